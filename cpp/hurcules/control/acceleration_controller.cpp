@@ -298,8 +298,10 @@ void AccelerationController::fill_rates(std::size_t k) {
       lower.setConstant(-kInfinity);
       upper.setConstant(kInfinity);
     } else if (task->commands_acceleration()) {
-      lower.setZero();
-      upper.setZero();
+      // an interval, as of torques, says nothing of rates
+      const auto free = (task->lower().array() < task->upper().array());
+      upper = free.select(Vector::Constant(rows, kInfinity), 0.0);
+      lower = -upper;
     } else if (task->is_limit()) {
       limit_rates(*task, rates_, lower, upper);
     } else {

@@ -66,17 +66,26 @@ void ContactForces::place(StackProblem& problem) {
   problem.bounds().lower.tail(size_).setZero();
   problem.bounds().upper.tail(size_).setConstant(std::numeric_limits<double>::infinity());
   const std::vector<StackLevel>& levels = problem.stack().levels();
-  level_ = 0;
-  while (levels[level_].limits || levels[level_].tasks.front() != &torques_) ++level_;
+  places_.clear();
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    Index row = 0;
+    for (const Task* task : levels[k].tasks) {
+      if (const auto* limits = dynamic_cast<const TorqueLimits*>(task))
+        places_.push_back({k, row, limits});
+      row += task->rows();
+    }
+  }
 }
 
 void ContactForces::fill(Hierarchy& hierarchy) const {
   if (size_ == 0) return;
-  Matrix& A = hierarchy[level_].A;
-  Index column = n_;
-  for (const ContactTask* contact : contacts_) {
-    A.middleCols(column, contact->edges()) = -contact->efforts();  // E lambda / (m g)
-    column += contact->edges();
+  for (const auto& [level, row, limits] : places_) {
+    Index column = n_;
+    for (const ContactTask* contact : contacts_) {
+      hierarchy[level].A.block(row, column, n_, contact->edges()).noalias() =
+          -unit_ * limits->weights().asDiagonal() * contact->efforts();
+      column += contact->edges();
+    }
   }
   hierarchy.back().A.rightCols(size_).setIdentity();
 }

@@ -6,7 +6,8 @@
 //   contacts          J qddot + Jdot qdot = -L J qdot                  they yield to torque limits
 //   ... the stack's own levels ...
 //   least forces      lambda = 0, as near as what is above leaves: it spreads the load
-// The torque limits come before the level of the stack that has contacts. Forces are
+// The torque limits come before the level of the stack that has contacts; those of one's own count
+// the forces wherever they are. Forces are
 // counted in the robot's weight, so that regularisation weighs them beside accelerations.
 #pragma once
 
@@ -60,7 +61,13 @@ class ContactForces {
   TorqueLimits torques_;
   std::optional<LeastForces> least_;
   std::vector<const ContactTask*> contacts_;
-  std::size_t level_ = 0;  // of the torque limits, in the problem
+  // rows of torque limits in the problem
+  struct Place {
+    std::size_t level;
+    Index row;
+    const TorqueLimits* limits;
+  };
+  std::vector<Place> places_;
   Index size_ = 0;
   Vector lambda_;  // [N] (f)
 };

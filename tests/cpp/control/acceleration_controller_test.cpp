@@ -182,6 +182,26 @@ TEST_F(Acceleration, KeepsTorquesWithinTheirLimits) {
   EXPECT_LT(excess, 1e-6);
 }
 
+TEST_F(Acceleration, ArrivesBelowTorqueLimits) {
+  TorqueLimits torque("torque", robot_);
+  const Vector limit = (Vector(7) << 50, 60, 20, 15, 4, 4, 2).finished();
+  torque.set_interval(-limit, limit);
+  Vector tau(robot_.size());
+  for (const bool first : {true, false}) {
+    AccelerationController dynamic(robot_);
+    dynamic.set_stack(first ? Stack({joint_, torque, hand_, posture_})
+                            : Stack({joint_, hand_, torque, posture_}));
+    hand_.set_target(hand_.target() + Vector3(0.0, 0.05, first ? 0.05 : -0.05));
+    for (int i = 0; i < 4000; ++i) {
+      tick(dynamic);
+      robot_.inverse_dynamics(dynamic.acceleration(), tau);
+      ASSERT_LE((tau.cwiseAbs() - limit).maxCoeff(), 1e-6) << "tick " << i;
+    }
+    hand_.update(robot_);
+    EXPECT_LT(hand_.error().norm(), 1e-4);
+  }
+}
+
 TEST_F(Acceleration, SpeedFadesWhereTheArmIsOutstretched) {
   // K08: the hand is led beyond its reach; speeds and accelerations stay small, and fall
   AccelerationControllerOptions options;

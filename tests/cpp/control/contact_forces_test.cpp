@@ -94,6 +94,29 @@ TEST_F(Contacts, AreTheRateOfMomentumInsideTheirCones) {
   }
 }
 
+TEST_F(Contacts, CountInTorqueLimitsOfOnesOwn) {
+  TorqueLimits limits("own", robot_);
+  const StackLevel own("own", {&limits}, 0.0);  // unregularised, as the stack's own
+  for (const Stack& stack :
+       {own < contacts() < com_ < posture_, contacts() < own < com_ < posture_,
+        contacts() < com_ < posture_ < own}) {
+    AccelerationController controller(robot_, {.max_acceleration = 200.0});
+    controller.set_stack(stack);
+    EXPECT_TRUE(near(controller.compute(robot_), Vector::Zero(robot_.size()), 1e-6));
+    EXPECT_TRUE(near(carried(controller), Vector3(0, 0, 9.81 * mass_), 1e-6));
+  }
+  // a knee that gives less than it bears yields, and the others take over
+  Vector most = limits.upper();
+  const Index knee = robot_.coordinate("FL_knee");
+  controller_.set_stack(contacts() < com_ < trunk_ < posture_);
+  controller_.compute(robot_);
+  most[knee] = 0.5 * std::abs(torque(controller_)[knee]);
+  limits.set_interval(-most, most);
+  controller_.set_stack(own < contacts() < com_ < trunk_ < posture_);
+  controller_.compute(robot_);
+  EXPECT_LE(std::abs(torque(controller_)[knee]), most[knee] + 1e-6);
+}
+
 TEST_F(Contacts, TellWhatFrictionForbids) {
   com_.set_max_speed(50.0);
   com_.set_gain(20.0);
