@@ -220,3 +220,17 @@ def test_joints_that_are_held_are_told_unless_they_were_chosen_or_have_springs()
         hurcules.Robot(model, joints=["a"])
         springs = text.replace('name="b"/>', 'name="b" stiffness="50"/>')
         assert "b" in hurcules.Robot(mujoco.MjModel.from_xml_string(springs)).left_out
+
+
+def test_tendons_that_drive_and_their_limits_are_told() -> None:
+    tendon = '<tendon><fixed name="t" range="-1 1"><joint joint="b" coef="1"/></fixed></tendon>'
+    text = ARM.format(actuators=MOTORS.split("/>")[0] + "/>", ground=0)
+    text = text.replace('name="b"/>', 'name="b" stiffness="50"/>')
+    text = text.replace("<actuator>", tendon + "<actuator>")
+    pulled = text.replace("</actuator>", '<motor tendon="t"/></actuator>')
+    with pytest.warns(UserWarning, match="of their own drives are held: b;"):
+        hurcules.Robot(mujoco.MjModel.from_xml_string(pulled))
+    model = mujoco.MjModel.from_xml_string(text)
+    assert "Tendons" not in hurcules.Robot(model).left_out  # b is held: it does not move
+    both = hurcules.Robot(model, joints=["a", "b"])
+    assert both.left_out == "Tendons whose limits of length are not kept: t"

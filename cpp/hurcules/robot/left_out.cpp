@@ -42,7 +42,7 @@ class Kept {
     std::vector<std::string> names;
     for (int j = 0; j < m_.njnt; ++j) {
       if (m_.jnt_type[j] == mjJNT_FREE || has(j)) continue;
-      if (!all && (m_.jnt_stiffness[j] != 0.0 || carries(j))) continue;
+      if (!all && ((m_.jnt_stiffness[j] != 0.0 && !pulled(j)) || carries(j))) continue;
       if (moves(m_.jnt_bodyid[j])) names.push_back(name_or_number(m_, mjOBJ_JOINT, j));
     }
     return names;
@@ -52,6 +52,14 @@ class Kept {
     std::vector<std::string> names;
     for (int i = 0; i < m_.neq; ++i)
       if (m_.eq_active0[i] && !keeps(i)) names.push_back(constraint_name(m_, i));
+    return names;
+  }
+
+  // whose limits of length the coordinates do not keep
+  [[nodiscard]] std::vector<std::string> tendons() const {
+    std::vector<std::string> names;
+    for (int t = 0; t < m_.ntendon; ++t)
+      if (m_.tendon_limited[t] && turns(t)) names.push_back(name_or_number(m_, mjOBJ_TENDON, t));
     return names;
   }
 
@@ -70,6 +78,38 @@ class Kept {
   [[nodiscard]] bool carries(int joint) const {
     for (const CarryingJoint& one : carrying_joints(robot_))
       if (one.dof == m_.jnt_dofadr[joint]) return true;
+    return false;
+  }
+  // an actuator drives it by a fixed tendon
+  [[nodiscard]] bool pulled(int joint) const {
+    for (int a = 0; a < m_.nu; ++a) {
+      if (m_.actuator_trntype[a] != mjTRN_TENDON) continue;
+      const int tendon = m_.actuator_trnid[2 * a], first = m_.tendon_adr[tendon];
+      for (int w = first; w < first + m_.tendon_num[tendon]; ++w)
+        if (m_.wrap_type[w] == mjWRAP_JOINT && m_.wrap_objid[w] == joint) return true;
+    }
+    return false;
+  }
+  // a fixed tendon by its joints, a spatial one by the trees that its sites and geoms are on
+  [[nodiscard]] bool turns(int tendon) const {
+    const int first = m_.tendon_adr[tendon];
+    for (int w = first; w < first + m_.tendon_num[tendon]; ++w) {
+      const int id = m_.wrap_objid[w];
+      switch (m_.wrap_type[w]) {
+        case mjWRAP_JOINT:
+          if (has(id)) return true;
+          break;
+        case mjWRAP_SITE:
+          if (moves(m_.site_bodyid[id])) return true;
+          break;
+        case mjWRAP_SPHERE:
+        case mjWRAP_CYLINDER:
+          if (moves(m_.geom_bodyid[id])) return true;
+          break;
+        default:
+          break;
+      }
+    }
     return false;
   }
   [[nodiscard]] bool has(int joint) const { return joints_[static_cast<std::size_t>(joint)]; }
@@ -110,6 +150,10 @@ std::vector<std::string> unkept_constraints(const Robot& robot) {
   return Kept(robot).constraints();
 }
 
+std::vector<std::string> unkept_tendon_limits(const Robot& robot) {
+  return Kept(robot).tendons();
+}
+
 std::string held_joints(const Robot& robot) {
   if (names_coordinates(*robot.model())) return "";
   const std::vector<std::string> joints = Kept(robot).joints(false);
@@ -138,6 +182,10 @@ std::string left_out(const Robot& robot) {
     text += std::string(text.empty() ? "" : ". ") +
             "Constraints of the model that the coordinates do not keep: " + listed(constraints) +
             "; where joints=[...] names as many as they leave free, the others follow";
+  }
+  if (const std::vector<std::string> tendons = unkept_tendon_limits(robot); !tendons.empty()) {
+    text += std::string(text.empty() ? "" : ". ") +
+            "Tendons whose limits of length are not kept: " + listed(tendons);
   }
   return text;
 }
