@@ -60,9 +60,9 @@ class Drive(Environment):
     | 1     | drive_yaw_rate | rad/s | 1.0   | yaw rate, > 0 to the left                        |
     | 2     | legs           | rad/s | 0.3   | both knees: > 0 lifts the body on its lower legs |
 
-    On flat ground (`safe`), legs keep away from the arms. While its knees are beyond 0.05 rad it
-    drives at 0.5 m/s and 0.5 rad/s at most, and they turn only below 0.6 m/s, so that it does not
-    tip over.
+    On flat ground (`safe`), legs keep away from the arms, and it does not tip over: while its knees
+    are beyond 0.02 rad it drives at 0.5 m/s and 0.5 rad/s at most and gains or loses 1 m/s^2, and
+    they turn only below 0.6 m/s; within 0.1 rad they fold where it is to drive faster.
 
     Where it climbs, legs are straight at a knee of pi, and < 0 lifts the upper ones, which lead;
     the trunk turns with the knees, so that it stays leant over the lower legs.
@@ -429,9 +429,10 @@ class Drive(Environment):
     def command(self, action: Mapping[str, Array], numbers: Numbers) -> Mapping[str, Array]:
         """`steady`; where it climbs, the trunk turns with the knees: leant over the lower legs."""
         if self.safe:
-            knee, speed = numbers["q/KN"], np.linalg.norm(numbers["velocity/upper_legs"], axis=1)
+            knee, forward = numbers["q/KN"], self.goals(numbers)[0][:, 2:]
+            speed = _into(forward, numbers["velocity/upper_legs"][:, :2])[:, 0]
             legs = action.get("legs", np.zeros_like(knee))
-            drive, legs = steady(action["drive"], legs, knee, speed)
+            drive, legs = steady(action["drive"], legs, knee, speed, numbers.dt)
             return {**action, "drive": drive} | ({"legs": legs} if "legs" in action else {})
         if not self._climbs or "legs" not in action:
             return action

@@ -145,6 +145,10 @@ class Numbers:
             view.flags.writeable = False
         return view
 
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a quantity or entry of the memory of this name."""
+        return name in self._places or name in self.memory
+
     def row(self, *names: str) -> Array:
         """Several of them side by side, (n, ...); not to be written to."""
         run = self._places.run(names)

@@ -6,6 +6,7 @@ import copy
 import reprlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
@@ -28,7 +29,7 @@ from hurcules_envs.checks import (
     require_unchanged,
     warn_of_still_things,
 )
-from hurcules_envs.copies import GENERATOR, generator_numbers, generator_state
+from hurcules_envs.copies import GENERATOR, generator_numbers, generator_state, model_number
 from hurcules_envs.environment import Array, Environment, Numbers, Places, Start
 from hurcules_envs.randomisation import TOLD, Randomisation
 
@@ -288,10 +289,14 @@ class Episodes:
         self._kept = _Kept(names, drawn | self._info)
         return self._kept
 
+    @cached_property
+    def _model_number(self) -> float:
+        return model_number(self.environment.simulation.model)
+
     def state(self) -> Array:
         """(n, s) everything that decides how the episodes go on."""
-        rate = np.full((self.n, 1), self.environment.rate)
-        parts = [rate, self.batch.state(), self._action, self._worst[:, None]]
+        made = np.tile([self.environment.rate, self._model_number], (self.n, 1))
+        parts = [made, self.batch.state(), self._action, self._worst[:, None]]
         parts += [np.stack([generator_numbers(one) for one in self.generators])]
         parts += [self.randomisation.state(self._action.shape[1])]
         parts += [self.memory[name] for name in self.memory]
@@ -311,11 +316,11 @@ class Episodes:
         seen = self._read().copy()
         rest += seen.shape[1]
         own = self.batch.state().shape[1]
-        values = state_of(state, (self.n, 1 + own + rest))
+        values = state_of(state, (self.n, 2 + own + rest))
         # of what was read one may be NaN: the margin of a robot that cannot tip
         require_no_nan("state", values[:, : -seen.shape[1]])
         chosen = np.ones(self.n, dtype=bool) if mask is None else mask
-        rates, values = values[chosen, 0], values[:, 1:]
+        (rates, models), values = values[chosen, :2].T, values[:, 2:]
         place = own + self._action.shape[1] + 1
         generators = {
             int(i): generator_state(values[i, place : place + GENERATOR])
@@ -325,6 +330,10 @@ class Episodes:
             raise hurcules.Error(
                 f"state: wanted one of rate={self.environment.rate:g} Hz, "
                 f"got one of {rates[other][0]:g} Hz"
+            )
+        if (models != self._model_number).any():
+            raise hurcules.Error(
+                "state: wanted one of this model, got one of another robot, ground or fidelity"
             )
         self.batch.restore(values[:, :own], chosen.tolist())
         for episode, numbers in generators.items():
@@ -473,6 +482,10 @@ class Episodes:
             raise hurcules.Error(
                 f"compute_reward: wanted achieved and desired of one shape (..., {goal}), "
                 f"got {one} and {other}"
+            )
+        if not isinstance(info, Mapping) and info and (len(info),) != one[:-1]:
+            raise hurcules.Error(
+                f"compute_reward: wanted an info for each goal, got {len(info)} for {one[:-1]}"
             )
         return self.environment.compute_reward(achieved, desired, info)
 

@@ -126,7 +126,9 @@ def load_robot(
         return _hurcules(robot)
     if not Path(robot).is_file():
         known = ", ".join(hurcules.models.names())
-        raise hurcules.Error(f"robot: wanted {known} or the path of a model, got {robot!r}")
+        raise hurcules.Error(
+            f"robot: wanted {known} or the path of a model, got {robot!r}: no such file"
+        )
     if not frames or not 1 <= len(frames) <= 2 or len(set(frames)) < len(frames):
         raise hurcules.Error(
             f"robot: {robot} wants frames=(...), --frame in a shell, the names of its one or two "

@@ -246,7 +246,12 @@ class SingleEnv(gymnasium.Env[Any, NDArray[np.float32]], Copied, Ranged):
         self._over = False
 
     def observe(self, *, noise: bool = True) -> Observation:
-        """The observation now, after `set_state` say; without noise what a critic may know."""
+        """The observation now, after `set_state` say; without noise what a critic may know.
+
+        Raises:
+            gymnasium.error.ResetNeeded: no episode has begun.
+        """
+        self._require_begun("observe")
         return self._seen(self._episodes.observe(noise=noise))
 
     def render(self) -> NDArray[np.uint8] | None:

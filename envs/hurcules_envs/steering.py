@@ -8,25 +8,33 @@ from hurcules_envs.environment import Array
 
 __all__ = ["along", "steady", "to_pose"]
 
-FOLDED = 0.05  # [rad] of the knees, within which both tracks of a leg lie on the ground
+FOLDED = 0.02  # [rad] of the knees, within which both tracks of a leg lie on the ground
 SLOW = 0.5  # [m/s], [rad/s] of the drive with its legs off the ground, or on their tips
+GENTLE = 1.0  # [m/s^2] there
+NEARLY, FOLDS = 0.1, 0.3  # [rad] of the knees, from where they fold for a faster drive; [rad/s]
 
 
-def steady(drive: Array, legs: Array, knee: Array, speed: Array) -> tuple[Array, Array]:
+def steady(drive: Array, legs: Array, knee: Array, speed: Array, dt: float) -> tuple[Array, Array]:
     """A drive and legs that do not tip the robot over on flat ground.
 
-    With its legs unfolded it drives slowly, and it moves them only when it is slow: half of its
-    support goes with them.
+    With its legs unfolded it drives slowly and changes its speed gently, and it moves them only
+    when it is slow: half of its support goes with them. Nearly folded they fold where it is to
+    drive faster.
 
     Args:
         drive: (n, 2) speed [m/s], yaw rate [rad/s].
         legs: (n, k) [rad/s] of the knees.
         knee: (n, 1) [rad].
-        speed: (n,) [m/s] of the robot.
+        speed: (n,) [m/s] of the robot along its heading.
+        dt: [s] until the next command.
     """
     slow = np.clip(drive, -SLOW, SLOW)
-    still = speed[:, None] < SLOW + 0.1
-    return np.where(np.abs(knee) < FOLDED, drive, slow), np.where(still, legs, 0.0)
+    slow[:, 0] = np.clip(slow[:, 0], speed - GENTLE * dt, speed + GENTLE * dt)
+    fast = (np.abs(drive) > SLOW).any(axis=1, keepdims=True)
+    legs = np.where(np.abs(speed[:, None]) < SLOW + 0.1, legs, 0.0)
+    fold = np.clip(-knee / dt, -FOLDS, FOLDS)
+    legs = np.where(fast & (np.abs(knee) < NEARLY), fold, legs)
+    return np.where(np.abs(knee) < FOLDED, drive, slow), legs
 
 
 def to_pose(goal: Array) -> tuple[Array, Array]:

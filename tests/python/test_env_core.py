@@ -132,6 +132,32 @@ def test_a_state_of_another_rate_is_refused(vector):
         made(10.0).set_state(made(20.0).get_state())
 
 
+def test_a_state_of_another_ground_is_refused():
+    def made(**options):
+        env = gym.make("Hurcules/Drive-v0", fidelity="fast", **options).unwrapped
+        env.reset(seed=0)
+        return env
+
+    ramps = made(terrain="ramps").get_state()
+    made(terrain="ramps").set_state(ramps)
+    for other in ({"terrain": "slope"}, {"terrain": "ramps", "terrain_seed": 2}):
+        with pytest.raises(hurcules.Error, match="wanted one of this model"):
+            made(**other).set_state(ramps)
+
+
+def test_numbers_say_what_is_in_them_and_rewards_want_as_many_infos_as_goals():
+    env = gym.make("Hurcules/Reach-v0", **FAST).unwrapped
+    with pytest.raises(ResetNeeded, match=r"before observe\(\)"):
+        env.observe()
+    env.reset(seed=0)
+    numbers = env._episodes.numbers
+    assert next(iter(env.environment.memory)) in numbers
+    assert "q/NO" not in numbers
+    goals = np.zeros((4, env.environment.goal))
+    with pytest.raises(hurcules.Error, match=r"wanted an info for each goal, got 3 for \(4,\)"):
+        env.compute_reward(goals, goals, [{}] * 3)
+
+
 def copied(env):
     return pickle.loads(pickle.dumps(env))
 

@@ -196,7 +196,7 @@ def test_its_twin_of_joints_climbs_too():
 
 
 def bang_bang(safe, steps=80):
-    """Four robots for so many steps at full speed with their legs up: (self-contacts, speeds)."""
+    """Four robots whose legs go up while they drive slowly, then full speed: (contacts, speeds)."""
     vector = gym.make_vec(
         DRIVE, num_envs=4, threads=1, fidelity="fast", safe=safe, autoreset_mode="Disabled"
     ).unwrapped
@@ -204,7 +204,8 @@ def bang_bang(safe, steps=80):
     contacts, speeds = 0, []
     for step in range(steps):
         turn = 1.0 if step // 5 % 2 else -1.0
-        action = np.tile(np.array([turn if step > 40 else 0.2, turn, 1.0], np.float32), (4, 1))
+        drive = [1.0, turn] if step > 40 else [0.2, 0.4 * turn]
+        action = np.tile(np.array([*drive, 1.0], np.float32), (4, 1))
         observation, _, _, _, info = vector.step(action)
         contacts += int((info["self_contacts"] > 0).sum())
         speeds.append(np.abs(observation["observation"][:, 4]).max())
@@ -227,6 +228,16 @@ def test_folded_it_drives_as_fast_as_without_the_levels():
         for _ in range(20):
             observation, *_ = env.step(np.array([1.0, 0.0, 0.0], np.float32))
         assert observation["observation"][4] == pytest.approx(1.5, abs=0.01)
+
+
+def test_legs_fold_where_it_is_to_drive_fast():
+    env = gym.make(DRIVE, fidelity="kinematic").unwrapped
+    env.reset(seed=0)
+    for legs, speed, knee in ((1.0, 0.3, 0.09), (1.0, 1.0, 0.0), (1.0, 0.3, 0.3), (1.0, 1.0, 0.6)):
+        for _ in range(round(abs(knee - env.observe()["observation"][13]) / 0.03)):
+            observation, *_ = env.step(np.array([speed, 0.0, legs], np.float32))
+        assert observation["observation"][13] == pytest.approx(knee, abs=0.03)
+        assert observation["observation"][4] < (1.6 if knee == 0.0 else 0.55)
 
 
 def test_safe_levels_are_those_of_flat_ground():
