@@ -1,7 +1,7 @@
 """Environments under actions without sense: what passes a limit, touches itself, the ground, falls.
 
-Four kinds of actions, in [-1, 1]: `uniform` and `bang-bang` (ends only) are drawn anew every half
-second, `sine` gives each number a frequency of 0.1 to 2 Hz of its own, `adversary` climbs: each
+Five kinds of actions, in [-1, 1]: `uniform`, `bang-bang` (ends only) and `mixed` (30, 50 or 100 % of
+an end) are drawn anew every half second, `sine` gives each number a frequency of 0.1 to 2 Hz of its own, `adversary` climbs: each
 quarter of a second it turns one number round, and takes that back where the nearest parts of the
 robot did not come nearer. Four layers: what the environment commands (twists of hands, forces, the
 drive) above the safe levels (distances from itself and the ground, balance) and above the limits
@@ -37,7 +37,7 @@ LAYERS: dict[str, tuple[str, dict[str, Any]]] = {
     "joints, safe levels": ("Joint", {"safe": True}),
     "joints, limits alone": ("Joint", {"safe": False}),
 }
-KINDS = ("uniform", "bang-bang", "sine", "adversary")
+KINDS = ("uniform", "bang-bang", "mixed", "sine", "adversary")
 
 
 class Actions:
@@ -55,7 +55,8 @@ class Actions:
     def _drawn(self, shape: tuple[int, ...]) -> Array:
         if self._kind == "uniform":
             return self._random.uniform(-1.0, 1.0, shape)
-        return self._random.choice([-1.0, 1.0], shape)
+        ends = self._random.choice([-1.0, 1.0], shape)
+        return ends * self._random.choice([0.3, 0.5, 1.0], shape) if self._kind == "mixed" else ends
 
     def next(self, nearest: Array) -> Array:
         """The actions of the next step; `nearest` (n,) [m] parts of each robot now."""

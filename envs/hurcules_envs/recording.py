@@ -20,7 +20,7 @@ import gymnasium
 import numpy as np
 
 import hurcules
-from hurcules.output import differing
+from hurcules.output import WriteError, differing
 from hurcules.validation import require_known
 from hurcules_envs.checks import require_whole
 from hurcules_envs.data_formats import FORMATS
@@ -159,7 +159,7 @@ def _told(target: Path, paths: Sequence[Path]) -> Iterator[None]:
     except (OSError, ImportError, RuntimeError) as error:  # the last is HDF5's word for the first
         reason = getattr(error, "strerror", None) or error
         told = f"{target} could not be written: {reason}. {_kept(paths)}"
-        raise hurcules.Error(told.strip()) from error
+        raise WriteError(told.strip()) from error
 
 
 def _kept(paths: Sequence[Path]) -> str:
