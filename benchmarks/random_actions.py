@@ -1,13 +1,13 @@
 """Environments under actions without sense: what passes a limit, touches itself, the ground, falls.
 
 Five kinds of actions, in [-1, 1]. `uniform`, `bang-bang` (ends only) and `mixed` (30, 50 or 100 %
-of an end) are drawn anew every half second. `sine` gives each number a frequency of 0.1 to 2 Hz of its
-own. `adversary` climbs: each quarter of a second it turns one number round, and takes that back
-where the nearest parts of the robot did not come nearer.
+of an end) are drawn anew every half second. `sine` gives each number a frequency of 0.1 to 2 Hz
+of its own. `adversary` climbs: each quarter of a second it turns one number round, and takes that
+back where the nearest parts of the robot did not come nearer.
 
 Four layers: what the environment commands (twists of hands, forces, the drive) above the safe
-levels (distances from itself and the ground, balance) and above the limits alone, and velocities of the
-joints above each.
+levels (distances from itself and the ground, balance) and above the limits alone, and velocities
+of the joints above each.
 
 Episodes of 20 s go on side by side until so many control ticks have been taken; one that is over
 begins anew.
