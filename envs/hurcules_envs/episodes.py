@@ -483,9 +483,10 @@ class Episodes:
                 f"compute_reward: wanted achieved and desired of one shape (..., {goal}), "
                 f"got {one} and {other}"
             )
-        if not isinstance(info, Mapping) and info and (len(info),) != one[:-1]:
+        infos = 0 if info is None or isinstance(info, Mapping) else len(info)
+        if infos > 1 and infos not in one[-2:-1]:
             raise hurcules.Error(
-                f"compute_reward: wanted an info for each goal, got {len(info)} for {one[:-1]}"
+                f"compute_reward: wanted an info for each goal, got {infos} for {one[:-1]}"
             )
         return self.environment.compute_reward(achieved, desired, info)
 

@@ -439,8 +439,8 @@ class Robot:
     derivative of the rotation vector: `add_step` goes from one to the other.
     It has its own mjData: asking it never disturbs a simulation. One thread asks one Robot.
     Warns (UserWarning) of joint ranges that look like radians read as degrees, or the other way round, and,
-    without `joints`, of joints that are held although no spring holds them; `left_out` says all that are held
-    and which constraints are not kept.
+    without `joints`, of joints that are held although a tendon drives them or no spring holds them; `left_out`
+    says all that are held, and which constraints and limits of tendons are not kept.
     A frame is the name of a site, body, camera or geom, looked for in this order. W is the world.
 
     Args:
